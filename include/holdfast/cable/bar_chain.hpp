@@ -13,20 +13,23 @@
 
 namespace holdfast {
 
-/// Tension T = EA (l − l₀)/l₀ (N) of an elastic bar. `reach` (m) is the vector from its left to its
-/// right node, l = |reach|, l₀ (m) the unstretched `length`, EA (N) the axial stiffness.
+/// Tension T = EA (l − l₀)/l₀ (N) of an elastic bar, < 0 in compression. `reach` (m) is the vector
+/// from the bar's left end to its right end, l = |reach| its length, l₀ (m) its unstretched
+/// `length` and EA (N) its axial stiffness.
 template <class Scalar>
 Scalar bar_tension(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return axial_stiffness * (reach.norm() - length) / length;
 }
 
-/// Force T n (N) of a bar on its left node: its tension T along the unit vector n = reach/|reach|.
+/// Force vector T n (N) of a bar on its left node. T is the tension by bar_tension(), with the same
+/// parameters, and n = reach/|reach| the unit vector towards the right node.
 template <class Scalar>
 Vector<Scalar, 2> bar_pull(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return reach * Scalar(axial_stiffness * (Scalar(1.0 / length) - Scalar(1) / reach.norm()));
 }
 
-/// Derivative (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of bar_pull() with respect to `reach`.
+/// Derivative matrix (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of the force bar_pull() with respect to
+/// `reach`. The symbols are those of bar_tension() and bar_pull(); I is the identity matrix.
 template <class Scalar>
 Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
                                 double axial_stiffness) {
@@ -38,19 +41,22 @@ Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
 
 /// A cable as a chain of N elastic bars and N + 1 nodes; the outer two nodes are the supports. The
 /// unstretched lengths of the bars add up to that of the cable. One node lies at the absorber. All
-/// bars left of this node are equally long, and so are all bars right of it. Each free node has the
-/// position [x, y]ᵀ (m) relative to the left support, y downward.
-/// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
+/// bars left of this node have equal unstretched lengths, and so have all bars right of it. The
+/// N − 1 nodes between the supports are free to move. A free node has the position [x, y]ᵀ (m)
+/// relative to the left support: x towards the right support, y downward. Free nodes and bars are
+/// numbered from 0, from left to right.
+/// @tparam Real  number type, always `double`; as a template the class is compiled only where used
 template <class Real>
 class BasicBarChain {
  public:
   /// Positions (m) or velocities (m/s) of the free nodes, one column per node.
   using Nodes = Eigen::Matrix<Real, 2, Eigen::Dynamic>;
 
-  /// @param conductor  conductor of the cable, one that `validate` accepts
-  /// @param position   distance x_p (m) of the absorber from the left support in the bare cable
+  /// @param conductor  admissible conductor of the cable, see `validate`
+  /// @param position   horizontal distance x_p (m) of the absorber from the left support in the
+  ///                   cable under its own weight alone, 0 < x_p < span
   /// @param elements   number N of bars, 2 … 10⁶
-  /// @throws InvalidParameter outside these ranges or unless 0 < x_p < span
+  /// @throws InvalidParameter for an argument outside its range
   BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
       : conductor_(checked(conductor, position, elements)),
         cable_(conductor),
@@ -68,21 +74,23 @@ class BasicBarChain {
   int elements() const { return static_cast<int>(lengths_.size()); }
   /// Number N − 1 of nodes between the supports.
   int free_nodes() const { return elements() - 1; }
-  /// Index of the free node at the absorber's place.
+  /// Index of the free node that carries the absorber, 0 … N − 2.
   int loaded_node() const { return loaded_node_; }
-  /// Unstretched length l₀ (m) of bar `element`, from free node `element` − 1 to `element`.
+  /// Unstretched length l₀ (m) of bar `element`, 0 … N − 1. The bar lies between the free nodes
+  /// `element` − 1 and `element`; the first and the last bar end at a support.
   Real length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
   /// Axial stiffness EA (N), the same for all bars.
   Real axial_stiffness() const { return cable_.axial_stiffness(); }
-  /// Conductor that the bars model.
+  /// Conductor whose cable the bars model.
   const Conductor<Real>& conductor() const { return conductor_; }
 
-  /// Lumped mass (kg) of a free node: half the mass of each of its two bars.
+  /// Lumped mass (kg) of free node `node`, 0 … N − 2: half the mass of each adjacent bar.
   Real mass(int node) const {
     return conductor_.mass_per_length * 0.5 * (length(node) + length(node + 1));
   }
 
-  /// Vector (m) from the left node of bar `element` to its right node; supports count as nodes.
+  /// Vector [x, y]ᵀ (m), y downward, from the left to the right end of bar `element`, 0 … N − 1, at
+  /// the positions `nodes` (m) of the free nodes.
   template <class Positions>
   auto reach(const Positions& nodes, int element) const {
     using Scalar = typename Positions::Scalar;
@@ -92,7 +100,7 @@ class BasicBarChain {
     return Vector<Scalar, 2>(to - from);
   }
 
-  /// Smallest tension (N) of all bars; zero or negative where a bar is slack.
+  /// Smallest tension (N) of all bars at the positions `nodes` (m); ≤ 0 if a bar is slack.
   Real smallest_tension(const Nodes& nodes) const {
     Real smallest = std::numeric_limits<Real>::infinity();
     for (int e = 0; e < elements(); ++e)
@@ -101,8 +109,9 @@ class BasicBarChain {
     return smallest;
   }
 
-  /// Positions (m) of the free nodes on the exact catenary under a load P (N, downward) at the
-  /// absorber, a first guess for the equilibrium of the bars; NaN if no catenary is found.
+  /// Positions (m) of the free nodes on the exact elastic catenary under gravity and a load P (N,
+  /// downward) at the absorber; NaN if no catenary is found. They are the start values of
+  /// chain_equilibrium().
   Nodes catenary_positions(Real load) const {
     const LoadedCable<Real> loaded = cable_.under_load(load, place_);
     Nodes nodes(2, free_nodes());
@@ -130,18 +139,20 @@ class BasicBarChain {
   std::vector<Real> lengths_;
 };
 
-/// The bar chain with numbers of type `double`.
+/// The bar chain BasicBarChain with numbers of type `double`.
 using BarChain = BasicBarChain<double>;
 
 /// Equilibrium of a bar chain.
 struct ChainEquilibrium {
   BarChain::Nodes nodes;       ///< positions (m) of the free nodes, valid if converged
   EquilibriumOutcome outcome;  ///< converged: forces balanced to round-off, every bar in tension
-  double unbalanced;           ///< largest component (N) of the unbalanced force at any node
+  double unbalanced;           ///< largest |component| (N) of the resultant force on a free node
 };
 
-/// Tangent stiffness ∂(internal force)/∂(positions) (N/m) of N bars: symmetric, block-tridiagonal,
-/// 2(N − 1) rows, x and y of each node in turn; positive definite where all bars are in tension.
+/// Tangent stiffness matrix (N/m) of N bars: the derivative of the internal forces on the free
+/// nodes with respect to their positions, at the positions `nodes` (m). It is symmetric and
+/// block-tridiagonal, and positive definite if all bars are in tension. Its 2(N − 1) rows and
+/// columns are ordered x₀, y₀, x₁, y₁ …
 template <class Real>
 Eigen::SparseMatrix<Real> tangent_stiffness(const BasicBarChain<Real>& chain,
                                             const typename BasicBarChain<Real>::Nodes& nodes) {
@@ -166,7 +177,8 @@ Eigen::SparseMatrix<Real> tangent_stiffness(const BasicBarChain<Real>& chain,
   return matrix;
 }
 
-/// Sum (N) of the forces on each free node: weight, pull of the bars, load P (N) at the absorber.
+/// Resultant force [x, y]ᵀ (N), y downward, on each free node at the positions `nodes` (m): the sum
+/// of the node's weight, the bars' forces and, at the absorber's node, `load` (N, downward).
 template <class Real>
 typename BasicBarChain<Real>::Nodes unbalanced_forces(
     const BasicBarChain<Real>& chain, const typename BasicBarChain<Real>::Nodes& nodes,
@@ -185,8 +197,8 @@ typename BasicBarChain<Real>::Nodes unbalanced_forces(
   return forces;
 }
 
-/// Equilibrium of the chain under gravity and a load P (N, downward) at the absorber's place:
-/// Newton's method from the exact catenary, each step halved until it reduces the unbalanced force.
+/// Equilibrium of the chain under gravity and a load P (N, downward) at the absorber's node, by
+/// Newton's method from the exact catenary. A step is halved until it reduces the resultant forces.
 /// @throws InvalidParameter for a load that is not finite
 template <class Real>
 ChainEquilibrium chain_equilibrium(const BasicBarChain<Real>& chain, double load) {

@@ -13,43 +13,41 @@
 
 namespace holdfast {
 
-/// Mass attached to a cable at the absorber's place.
+/// Masses attached to the cable's node at the absorber.
 struct HungMass {
-  double weight;          ///< mass (kg), ≥ 0, of which only the weight counts, not the inertia
-  double sideways = 0.0;  ///< mass (kg), ≥ 0, whose inertia counts along the span only
+  double weight;  ///< mass m (kg), ≥ 0, that has the weight m g but no inertia in the model
+  double sideways = 0.0;  ///< mass (kg), ≥ 0, that has inertia along the span only, and no weight
 };
 
-/// Distribution of a bar's mass on its two nodes. Each entry states the relative error of the wave
-/// speed at the wavenumber k (rad/m) with bars of length l (m).
+/// Mass matrix of a bar. Each entry states the relative error of the wave speed, at the wavenumber
+/// k (rad/m) with bars of length l (m).
 enum class BarMass {
-  lumped,    ///< half on each node, as in `CableElements`; waves are too slow by (kl)²/24
-  averaged,  ///< mean of the lumped and the consistent mass matrix; too slow by (kl)⁴/480
+  lumped,    ///< half the mass on each node, as in `CableElements`; waves too slow by (kl)²/24
+  averaged,  ///< mean of the lumped and the consistent mass matrix; waves too slow by (kl)⁴/480
 };
 
-/// The modes of a hanging cable with their shapes at the absorber's place.
+/// Result of cable_place_modes(): modes of a hanging cable with their shapes at the absorber. A
+/// bundle is one mode that replaces several high modes of the cable.
 struct CablePlaceModes {
-  EquilibriumOutcome outcome;            ///< outcome of the search for the equilibrium
-  std::vector<PlaceMode<double>> modes;  ///< modes by ascending ω; none without an equilibrium
-  int apart = 0;  ///< number of single modes before the first bundle of cable_place_modes()
+  EquilibriumOutcome outcome;            ///< whether the equilibrium was found
+  std::vector<PlaceMode<double>> modes;  ///< modes by ascending ω; empty without an equilibrium
+  int apart = 0;                         ///< number of modes below the first bundle
 };
 
 namespace detail {
 
-/// Lanczos' process on C⁻¹MC⁻ᵀ, with the stiffness K = CCᵀ and the masses M, started from C⁻¹e: Cᵀ
-/// times the deflection under a unit force e. The result is a tridiagonal matrix T (s²): the
-/// receptance is the static one times the (1, 1) entry of (I + s²T)⁻¹. Each vector is made
-/// orthogonal to its two predecessors first; what round-off leaves of the others is then small, and
-/// one pass over them is enough unless it changes the vector's length.
+/// Lanczos' process on C⁻¹MC⁻ᵀ, with the stiffness K = CCᵀ and the masses M, started from C⁻¹e with
+/// a unit force e. The result is a tridiagonal matrix T (s²): the receptance is the static one
+/// times the (1, 1) entry of (I + s²T)⁻¹. Each vector is made orthogonal to its two predecessors,
+/// then to all: one pass is enough unless it changes the vector's length.
 template <class Real>
 class FlexibilityLanczos {
  public:
   using Column = Vector<Real, Eigen::Dynamic>;
   using Square = Matrix<Real, Eigen::Dynamic>;
 
-  /// @param stiffness  K (N/m), positive definite
-  /// @param masses     M (kg)
-  /// @param degree     index of the degree of freedom on which the force acts
-  /// @param steps      size of T; T is smaller if the force excites fewer modes
+  /// @param degree  index of the degree of freedom on which the force acts
+  /// @param steps   size of T; T is smaller if the force excites fewer modes
   FlexibilityLanczos(const Eigen::SparseMatrix<Real>& stiffness,
                      const Eigen::SparseMatrix<Real>& masses, Eigen::Index degree,
                      Eigen::Index steps)
@@ -136,24 +134,24 @@ inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vect
 
 }  // namespace detail
 
-/// The modes of an undamped hanging cable about its equilibrium with the absorber's weight, with
-/// their vertical shapes φ_n at the absorber's node. They approximate the receptance of this node:
+/// Modes of an undamped hanging cable about its equilibrium with the weight on the absorber's node.
+/// The angular frequencies ω_n (rad/s) and the vertical shapes φ_n at this node, for modal masses
+/// of 1 kg, approximate the vertical receptance H (m/N) of the node at the complex frequency s:
 ///
 ///     H(s) = eᵀ (K + s²M)⁻¹ e ≈ Σ φ_n² / (s² + ω_n²).
 ///
-/// K is the tangent stiffness of the bars. M is their mass matrix, with `hung.sideways` at the
-/// node. e is the vertical unit vector of the node. Lanczos' process of `steps` steps makes the
-/// first 2·`steps` coefficients of H in powers of s² exact. Slow modes are found one by one.
-/// Several fast modes are replaced by one, a bundle. A mode is single if its residual in the
-/// process is below 10⁻⁷/ω_n². The damping ratio of a bundle is half its relative bandwidth; no
-/// wave then returns to the node. Modes that leave the absorber's node at rest do not appear. Work:
-/// O(bars · steps²).
-/// @tparam Real  `double`; a parameter so that the function is compiled only where it is used
+/// K is the tangent stiffness and M the mass matrix of the bars; M includes `hung.sideways`. e is
+/// the vertical unit vector at the node. A Lanczos process of `steps` steps reproduces the first
+/// 2·`steps` coefficients of H in powers of s². The lowest results are modes of the cable. A higher
+/// result may be a bundle: one mode that replaces several modes of the cable. It is a bundle if its
+/// Lanczos residual is at least 10⁻⁷/ω_n². Its damping ratio is half its relative bandwidth, so
+/// that no wave returns to the node. Modes with φ_n = 0 are left out. Work: O(bars · steps²).
+/// @tparam Real  number type, always `double`; as a template it is compiled only where used
 /// @param chain  the cable's bars, at least six per shortest wavelength of interest
-/// @param hung   mass on the absorber's node
+/// @param hung   masses on the absorber's node
 /// @param steps  number of Lanczos steps, 1 … 2(N − 1) for N bars
-/// @param mass   distribution of the bars' mass on the nodes
-/// @throws InvalidParameter for a negative mass, or steps outside this range
+/// @param mass   mass matrix of the bars
+/// @throws InvalidParameter for a negative mass, or a number of steps outside its range
 template <class Real>
 CablePlaceModes cable_place_modes(const BasicBarChain<Real>& chain, const HungMass& hung, int steps,
                                   BarMass mass = BarMass::averaged) {

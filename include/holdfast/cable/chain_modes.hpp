@@ -10,19 +10,19 @@
 
 namespace holdfast {
 
-/// One undamped in-plane mode of a cable in finite elements.
+/// One undamped in-plane mode of a cable that is modelled by finite elements.
 struct ElementsMode {
-  ModeFamily family;      ///< symmetry of the vertical displacement about mid-span
-  double frequency;       ///< natural frequency (Hz)
-  double along_share;     ///< share of the kinetic energy in motion along the span, 0 … 1
-  Eigen::VectorXd shape;  ///< displacements x, y of each free node, largest magnitude 1
+  ModeFamily family;   ///< symmetry of the vertical displacement about mid-span
+  double frequency;    ///< natural frequency (Hz)
+  double along_share;  ///< fraction of the kinetic energy in motion along the span, 0 … 1
+  Eigen::VectorXd shape;  ///< x₀, y₀, x₁, y₁ … displacements of the free nodes, largest magnitude 1
 };
 
-/// Undamped modes of the bare cable about its equilibrium.
+/// Undamped modes of a cable without absorber about its equilibrium.
 struct ElementsModes {
-  EquilibriumOutcome outcome;  ///< outcome of the search for the equilibrium
-  /// Modes in ascending order of frequency, both transverse and longitudinal ones, which
-  /// `along_share` distinguishes. Empty without an equilibrium.
+  EquilibriumOutcome outcome;  ///< whether the equilibrium was found
+  /// Transverse and longitudinal modes (`along_share` near 0 or near 1) in ascending order of
+  /// frequency. Empty without an equilibrium.
   std::vector<ElementsMode> modes;
 };
 
@@ -39,11 +39,10 @@ inline ModeFamily family_of(const Eigen::VectorXd& shape) {
 
 }  // namespace detail
 
-/// The `count` lowest undamped modes of the bare cable, modelled by N = `elements` equal bars:
+/// The `count` lowest undamped modes of a cable without absorber, with N = `elements` equal bars:
 /// K φ = ω² M φ with the tangent stiffness K at the equilibrium and the lumped masses M. Lumping
-/// makes the frequencies too low. K is stored dense: N up to about 1000 is practical.
-/// @throws InvalidParameter for an inadmissible conductor, an odd N, N < 2, or a count outside
-/// 1 … 2(N − 1)
+/// makes the frequencies too low. K is stored as a dense matrix: N up to about 1000 is practical.
+/// @throws InvalidParameter for an inadmissible conductor, N not 2, 4, 6 …, count not 1 … 2(N − 1)
 template <class Real>
 ElementsModes elements_modes(const Conductor<Real>& conductor, int elements, int count) {
   using Square = Matrix<Real, Eigen::Dynamic>;

@@ -11,16 +11,16 @@
 
 namespace holdfast {
 
-/// Stress–strain curves of the wires of one material in a conductor. A stress σ (Pa) is the wires'
-/// force over the area of the whole conductor. A strain ε is mechanical: it excludes thermal
-/// expansion and is 0 in the unloaded conductor at the reference temperature.
+/// Stress–strain curves σ = a₀ + a₁ε + … + a₄ε⁴ of one material's wires in a conductor. The stress
+/// σ (Pa) is the wires' force over the area of the whole conductor. The strain ε is mechanical: it
+/// excludes thermal expansion and is 0 in the unloaded conductor at the reference temperature.
 struct WireCurves {
-  std::array<double, 5> initial{};  ///< a₀ … a₄ of σ = Σ a_k ε^k (Pa): new, loaded for one hour
-  std::array<double, 5> creep{};  ///< a₀ … a₄ of σ = Σ a_k ε^k (Pa): after ten years of creep
-  double modulus = 0.0;           ///< slope dσ/dε (Pa) of unloading, ≥ 0; 0: no such wires
-  double expansion = 0.0;         ///< coefficient of thermal expansion α (1/K)
+  std::array<double, 5> initial{};  ///< a₀ … a₄ (Pa) of new wires that are loaded for one hour
+  std::array<double, 5> creep{};    ///< a₀ … a₄ (Pa) after ten years of creep
+  double modulus = 0.0;             ///< slope dσ/dε (Pa) on unloading, ≥ 0; 0: no such wires
+  double expansion = 0.0;           ///< coefficient of thermal expansion α (1/K)
 
-  /// Stress (Pa) at a strain on the curve `initial` or `creep`; 0 where the wires are slack.
+  /// Stress σ (Pa) of the curve `initial` or `creep` at a strain ε; 0 if the wires are slack.
   static double on(const std::array<double, 5>& curve, double strain) {
     if (strain <= 0.0) return 0.0;
     double stress = 0.0;
@@ -29,9 +29,9 @@ struct WireCurves {
   }
 };
 
-/// Wires that stretch linearly and never creep.
-/// @param modulus    E (Pa) of the wires times their share of the conductor's area, ≥ 0
-/// @param expansion  α (1/K)
+/// Curves of linearly elastic wires that do not creep.
+/// @param modulus    Young's modulus (Pa) times the wires' fraction of the conductor's area, ≥ 0
+/// @param expansion  coefficient of thermal expansion α (1/K)
 inline WireCurves linear_wires(double modulus, double expansion) {
   return {{0.0, modulus}, {0.0, modulus}, modulus, expansion};
 }
@@ -42,7 +42,7 @@ struct ConductorCurves {
   WireCurves core;                      ///< curves of the core; modulus 0: no core
   double reference_temperature = 20.0;  ///< temperature (°C) at which both materials are unstressed
   double largest_strain = 0.01;         ///< largest strain for which the curves are valid
-  bool creeps = false;                  ///< whether the initial and creep curves differ
+  bool creeps = false;                  ///< whether creep and load leave a permanent strain
 };
 
 /// Stress–strain curves of ACSR conductors of 26 aluminium and 7 steel wires, such as "Drake".
@@ -74,17 +74,17 @@ struct SpanWeather {
   double weight_per_length;  ///< load w (N/m) across the chord: conductor, ice and wind, > 0
 };
 
-/// Tension of a span in one weather.
+/// Tension, sag and strain of a span at one temperature and load, see SpanWeather.
 struct SpanTension {
   double horizontal;   ///< horizontal tension H (N)
-  double support;      ///< largest tension H cosh(wL/2H) (N), at the supports of the span L
+  double support;      ///< largest tension H cosh(wL/2H) (N), at the supports; L (m) is the span
   double sag;          ///< sag (H/w)(cosh(wL/2H) − 1) (m), in the plane of the load w
-  double core_share;   ///< core's share of the force, 0 … 1
-  double strain;       ///< mechanical strain of outer wires or core, whichever is larger
+  double core_share;   ///< fraction of the force that the core carries, 0 … 1
+  double strain;       ///< larger mechanical strain of outer wires and core, see WireCurves
   bool within_curves;  ///< whether the stress–strain curves are valid at `strain`
 };
 
-/// Sag H/w (cosh(wL/2H) − 1) (m) of a catenary of tension H (N), weight w (N/m) and span L (m).
+/// Sag (H/w)(cosh(wL/2H) − 1) (m) of a catenary of span L (m), weight w (N/m), tension H (N).
 inline double catenary_sag(double horizontal_tension, double weight_per_length, double span) {
   const double half = std::sinh(weight_per_length * span / (4.0 * horizontal_tension));
   return 2.0 * horizontal_tension / weight_per_length * half * half;
@@ -94,31 +94,31 @@ inline double catenary_sag(double horizontal_tension, double weight_per_length, 
 struct Stringing {
   SpanWeather weather;        ///< weather during the measurement
   double horizontal_tension;  ///< measured horizontal tension H (N), > 0
-  bool is_final = false;      ///< whether H was measured after creep and heaviest load
-  std::optional<SpanWeather> heaviest = {};  ///< heaviest load so far; none: creep alone counts
+  bool is_final = false;      ///< whether H was measured after ten years of creep and `heaviest`
+  std::optional<SpanWeather> heaviest = {};  ///< heaviest load so far; none: only creep acts
 };
 
 /// The change of state of a strung span: its tension at every temperature and load, when new and
 /// after ten years of creep and the heaviest load.
 ///
-/// The conductor has the unstressed length L₀. Under the load w and the horizontal tension H its
-/// catenary has the length S = (2H/w) sinh(wL/2H) and the strain ε = S/L₀ − 1. At the temperature T
-/// the stresses balance the mean tension:
+/// The conductor of unstressed length L₀ hangs in a span L. Under the load w and the horizontal
+/// tension H its catenary has the length S = (2H/w) sinh(wL/2H) and the strain ε = S/L₀ − 1. At the
+/// temperature T the stresses balance the mean tension:
 ///
 ///     A Σ_c σ_c(ε − α_c (T − T₀)) = H (L/2 + (H/2w) sinh(wL/H))/S
 ///
-/// The sum is over the outer wires and the core, A is the cross section of the conductor and T₀ the
-/// reference temperature. Slack wires have no stress. In a new conductor σ_c is the initial curve.
-/// Ten years of creep in the weather of the stringing leave a permanent strain in each material,
-/// and so does the heaviest load. At this strain the unloading line of slope `modulus` reaches
-/// zero. The final σ_c follows the line of the larger permanent strain, up to the initial curve. If
-/// `creeps` is false, no permanent strain remains. Source: experimental plastic elongation method;
+/// The sum is over the materials c: outer wires and core. A is the conductor's cross section, α_c
+/// the thermal expansion, T₀ the reference temperature. Slack wires have no stress. In a new
+/// conductor σ_c is the initial curve. Creep over ten years, in the weather of the measurement,
+/// leaves a permanent strain in each material. The heaviest load leaves one too; the larger counts.
+/// The final σ_c rises from zero at this strain with the slope `modulus`, up to the initial curve.
+/// Without `creeps` there is no permanent strain. Source: experimental plastic elongation method;
 /// CIGRE Technical Brochure 324, Sag-tension calculation methods for overhead lines, 2016.
 class StrungSpan {
  public:
   /// @param curves  stress–strain curves of the conductor
   /// @param area    cross section A (m²), > 0
-  /// @param span    span L (m), > 0; the ruling span where insulators swing between several spans
+  /// @param span    span L (m), > 0; the ruling span of several spans with swinging insulators
   /// @param stringing  measured tension, and the heaviest load so far
   /// @throws InvalidParameter naming the parameter that is out of range
   StrungSpan(const ConductorCurves& curves, double area, double span, const Stringing& stringing)
@@ -139,12 +139,12 @@ class StrungSpan {
     string_with(found * (1.0 - root(missing, 0.0, curves_.largest_strain)), stringing);
   }
 
-  /// Tension of the span when new, in a given weather.
+  /// Tension of the new span, without permanent strain, at a given temperature and load.
   SpanTension initial(const SpanWeather& weather) const {
     return tension(weather, horizontal_tension(weather, Law::initial), Law::initial);
   }
 
-  /// Tension of the span after creep and the heaviest load, in a given weather.
+  /// Tension after ten years of creep and the heaviest load, at a given temperature and load.
   SpanTension final(const SpanWeather& weather) const {
     return tension(weather, horizontal_tension(weather, Law::final), Law::final);
   }
@@ -153,7 +153,6 @@ class StrungSpan {
   enum class Law { initial, creep, final };
   static constexpr double longest_strain = 0.05;  // of a search
 
-  /// Zero of a function between two arguments.
   template <class Function>
   static double root(const Function& function, double lower, double upper) {
     const double at_lower = function(lower), at_upper = function(upper);
@@ -182,12 +181,10 @@ class StrungSpan {
     return outer_stress(strain, temperature, law) + core_stress(strain, temperature, law);
   }
 
-  /// Length S (m) of the catenary.
   double catenary_length(double horizontal, double weight) const {
     return 2.0 * horizontal / weight * std::sinh(weight * span_ / (2.0 * horizontal));
   }
 
-  /// Mean tension (N) along the catenary.
   double mean_tension(double horizontal, double weight) const {
     return horizontal *
            (span_ / 2.0 + horizontal / (2.0 * weight) * std::sinh(weight * span_ / horizontal)) /

@@ -8,26 +8,26 @@
 
 namespace holdfast {
 
-/// Model of the absorber on the continuous cable.
+/// Model of the absorber on a node of a cable that consists of elastic bars.
 enum class AbsorberReading {
-  weight,      ///< a weight without inertia
-  rigid_mass,  ///< a mass m₂ fixed to its node: inertia in both directions, Rayleigh damping α m₂
-  spring_mass,  ///< a mass below its node on a vertical spring and a vertical damper
+  weight,      ///< the weight m₂ g without inertia
+  rigid_mass,  ///< a mass m₂ fixed to the node: inertia in both directions, Rayleigh damping α m₂
+  spring_mass,  ///< a mass m₂ below the node on a vertical spring and a vertical damper
 };
 
-/// The absorber on the continuous cable.
+/// The absorber on a node of a cable that consists of elastic bars.
 struct HangingAbsorber {
-  AbsorberReading reading;  ///< model, which decides which members below are used
+  AbsorberReading reading;  ///< model of the absorber
   double mass;              ///< mass m₂ (kg), ≥ 0; > 0 for `spring_mass`
-  double stiffness = 0.0;   ///< spring stiffness k₂ (N/m), used for `spring_mass` only
-  double damping = 0.0;     ///< damper coefficient c₂ (N s/m), used for `spring_mass` only
-  /// Clamp mass M_c (kg), ≥ 0, used for `spring_mass` only: inertia fixed to the node, no weight
+  double stiffness = 0.0;   ///< spring stiffness k₂ (N/m), > 0; used for `spring_mass` only
+  double damping = 0.0;     ///< damper coefficient c₂ (N s/m), ≥ 0; used for `spring_mass` only
+  /// Clamp mass M_c (kg), ≥ 0; used for `spring_mass` only. It adds inertia to the node, no weight
   double clamp_mass = 0.0;
-  bool sideways = false;  ///< whether m₂ of a spring–mass moves along the span with the node
+  bool sideways = false;  ///< whether m₂ of a `spring_mass` has inertia along the span too
 };
 
-/// Refuses an absorber outside the ranges that its members state.
-/// @throws InvalidParameter for m₂ or M_c < 0; for the spring–mass also m₂ or k₂ ≤ 0, or c₂ < 0
+/// Rejects an absorber with a member outside its range.
+/// @throws InvalidParameter for m₂ or M_c < 0; for `spring_mass` also m₂ or k₂ ≤ 0, or c₂ < 0
 inline void validate(const HangingAbsorber& absorber) {
   require_non_negative("absorber mass m2", absorber.mass, "kg");
   require_non_negative("clamp mass", absorber.clamp_mass, "kg");
@@ -39,8 +39,8 @@ inline void validate(const HangingAbsorber& absorber) {
 
 /// Rayleigh damping: the damping matrix C = α M + β K of mass matrix M and stiffness matrix K.
 struct RayleighDamping {
-  double mass_factor;       ///< factor α of the masses (1/s), ≥ 0
-  double stiffness_factor;  ///< factor β of the stiffness (s), ≥ 0
+  double mass_factor;       ///< factor α of the mass matrix (1/s), ≥ 0
+  double stiffness_factor;  ///< factor β of the stiffness matrix (s), ≥ 0
 
   /// Damping ratio ζ = α/(2ω) + βω/2 of a mode of angular frequency ω (rad/s) > 0.
   double damping_ratio(double angular_frequency) const {
@@ -48,7 +48,7 @@ struct RayleighDamping {
   }
 };
 
-/// Rayleigh damping with the damping ratio ζ at the two frequencies ω₁/2π and ω₂/2π (Hz):
+/// Rayleigh damping that has the damping ratio ζ at two given frequencies, ω₁/2π and ω₂/2π (Hz):
 /// α = 2 ζ ω₁ω₂/(ω₁ + ω₂), β = 2 ζ/(ω₁ + ω₂).
 /// @throws InvalidParameter for ζ outside 0 … 1 or a frequency that is not positive
 inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequency,
@@ -62,29 +62,31 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
           2.0 * damping_ratio / (first + second)};
 }
 
-/// Equations of motion M v̇ + C v + f(q) = F of a cable as a chain of elastic bars, with absorber.
-/// q are positions, v velocities, M lumped masses, f internal forces, F loads. The damping matrix
-/// is C = α M + β K with the stiffness K at the equilibrium with the absorber's weight. The class
-/// computes the time derivative of the state and its Jacobian; it has no solver.
+/// Equations of motion M v̇ + C v + f(q) = F of a cable with an absorber. The cable is a chain of
+/// elastic bars, see BasicBarChain. q are positions, v velocities, M lumped masses, f internal
+/// forces, F loads. The damping matrix is C = α M + β K with the stiffness K at the equilibrium
+/// under gravity, absorber included. The class computes the time derivative of the state and the
+/// Jacobian of this derivative; it has no solver.
 ///
-/// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows the states of its
-/// node; a (m) is the absorber's drop from the equilibrium. The Jacobian is zero farther than
-/// `half_bandwidth()` from the diagonal. `push()` adds downward forces at the absorber.
-/// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
+/// The state is an array of states() numbers: [x, y, ẋ, ẏ] (m, m/s) of each free node in turn, x
+/// along the span, y downward. For a `spring_mass`, [a, ȧ] is inserted after the states of its
+/// node; a (m) is the absorber's downward displacement from the equilibrium.
+/// @tparam Real  number type, always `double`; as a template the class is compiled only where used
 template <class Real>
 class BasicCableElements {
  public:
   /// Positions (m) of the free nodes, one column per node.
   using Nodes = typename BasicBarChain<Real>::Nodes;
-  /// State vector of `states()` numbers.
+  /// State vector with `states()` entries.
   using States = Vector<Real, Eigen::Dynamic>;
 
   /// @param conductor  conductor of the cable, one that `validate` accepts
-  /// @param position   distance x_p (m) of the absorber from the left support, inside the span
+  /// @param position   horizontal distance x_p (m) of the absorber from the left support in the
+  ///                   cable under its own weight alone, 0 < x_p < span
   /// @param elements   number N of bars, 2 … 10⁶
   /// @param absorber   absorber on the node at x_p
   /// @param damping    damping of the cable; both factors ≥ 0
-  /// @throws InvalidParameter outside these ranges, or for an absorber that `validate` refuses
+  /// @throws InvalidParameter outside these ranges, or for an absorber that `validate` rejects
   BasicCableElements(const Conductor<Real>& conductor, Real position, int elements,
                      const HangingAbsorber& absorber, const RayleighDamping& damping)
       : chain_(conductor, position, elements), absorber_(absorber), damping_(damping) {
@@ -100,22 +102,22 @@ class BasicCableElements {
 
   /// The cable's bars and nodes, without absorber and damping.
   const BasicBarChain<Real>& chain() const { return chain_; }
-  /// Whether the absorber is a mass on a spring.
+  /// Whether the absorber is a `spring_mass`.
   bool is_sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
   /// Number of states of the differential equations.
   int states() const { return 4 * chain_.free_nodes() + (is_sprung() ? 2 : 0); }
-  /// Half-bandwidth of the Jacobian: 7, or 9 with the two further states of the spring–mass.
+  /// Half-bandwidth of the Jacobian, zero where |row − column| is larger: 7, or 9 if is_sprung().
   int half_bandwidth() const { return is_sprung() ? 9 : 7; }
 
-  /// Equilibrium with the absorber's weight.
+  /// Equilibrium of the cable under its own weight and the absorber's weight.
   const ChainEquilibrium& rest() const { return rest_; }
 
-  /// State at rest under a force in addition to the absorber's weight.
+  /// Result of held_by(): a state at rest under a static force.
   struct Start {
     States state;                ///< states() numbers with zero velocities; valid if converged
     EquilibriumOutcome outcome;  ///< converged: this equilibrium and rest() were both found
   };
-  /// State at rest under a force at the absorber's place in addition to the absorber's weight.
+  /// State at rest under a static force on the absorber's node, added to the absorber's weight.
   /// @param force  force (N), downward positive
   Start held_by(Real force) const {
     const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
@@ -130,16 +132,16 @@ class BasicCableElements {
     return start;
   }
 
-  /// Drop z of the absorber's node and drop a of the absorber from the equilibrium, with their
-  /// velocities: [z, ż, a, ȧ] (m, m/s, m, m/s); only with a spring–mass.
+  /// Motion [z, ż, a, ȧ] (m, m/s, m, m/s) at the absorber; for a `spring_mass` only. z and a are
+  /// the downward displacements of the absorber's node and of the absorber from the equilibrium.
   Vector<Real, 4> at_absorber(const Real* state) const {
     const int own = first_state(chain_.loaded_node());
     return {state[own + 1] - rest_.nodes(1, chain_.loaded_node()), state[own + 3], state[own + 4],
             state[own + 5]};
   }
 
-  /// Adds `node_velocity` (m/s) to the motion of the absorber's node, and `displacement` (m) and
-  /// `velocity` (m/s) to the absorber's motion, all downward; only with a spring–mass.
+  /// Adds `node_velocity` (m/s) to the velocity of the absorber's node. Adds `displacement` (m) and
+  /// `velocity` (m/s) to those of the absorber. All are downward. For a `spring_mass` only.
   void strike(Real* state, Real node_velocity, Real displacement, Real velocity) const {
     const int own = first_state(chain_.loaded_node());
     state[own + 3] += node_velocity;
@@ -147,21 +149,21 @@ class BasicCableElements {
     state[own + 5] += velocity;
   }
 
-  /// Adds to d(state)/dt the accelerations due to forces (N, downward) on the absorber's node and,
-  /// with a spring–mass, on the absorber.
+  /// Adds to `rate_of_state`, d(state)/dt, the accelerations by two downward forces: `on_node` (N)
+  /// on the absorber's node and, for a `spring_mass` only, `on_absorber` (N) on the absorber.
   void push(Real* rate_of_state, Real on_node, Real on_absorber) const {
     const int own = first_state(chain_.loaded_node());
     rate_of_state[own + 3] += on_node / inertia(chain_.loaded_node())[1];
     if (is_sprung()) rate_of_state[own + 5] += on_absorber / absorber_.mass;
   }
 
-  /// Drop (m) of the absorber's node from the equilibrium.
+  /// Downward displacement (m) of the absorber's node from the equilibrium rest().
   template <class State>
   auto displacement(const State& state) const {
     return state[first_state(chain_.loaded_node()) + 1] - rest_.nodes(1, chain_.loaded_node());
   }
 
-  /// Computes d(state)/dt for any number type; both arrays have states() numbers.
+  /// Computes `rate_of_state` = d(state)/dt; both arrays have states() numbers of any number type.
   template <class Scalar>
   void rate(const Scalar* state, Scalar* rate_of_state) const {
     // Each bar is computed once; its pull acts on its left node, and reversed on its right node.
@@ -186,7 +188,7 @@ class BasicCableElements {
     }
   }
 
-  /// Calls set(row, column, value) for every entry of ∂rate/∂state that can differ from zero.
+  /// Calls set(row, column, value) for each entry of ∂(d(state)/dt)/∂(state) that can be nonzero.
   template <class Set>
   void jacobian(const Real* state, Set&& set) const {
     const Nodes nodes = positions(state);
@@ -227,10 +229,10 @@ class BasicCableElements {
     }
   }
 
-  /// Smallest tension (N) of the bars; the model of the cable is valid while this is positive.
+  /// Smallest tension (N) of all bars; the model of the cable is valid while it is positive.
   Real margin(const Real* state) const { return chain_.smallest_tension(positions(state)); }
 
-  /// Positions (m) of the free nodes.
+  /// Positions [x, y]ᵀ (m) of the free nodes in a state.
   Nodes positions(const Real* state) const {
     Nodes nodes(2, chain_.free_nodes());
     for (int node = 0; node < chain_.free_nodes(); ++node)
@@ -259,7 +261,6 @@ class BasicCableElements {
       drag[1] *= chain_.mass(node) / inertia(node)[1];
     return drag;
   }
-  /// Position (m) and velocity (m/s) of a node.
   template <class Scalar>
   struct NodeMotion {
     Vector<Scalar, 2> place, velocity;
@@ -298,7 +299,6 @@ class BasicCableElements {
     rate_of_state[own + 5] = -spring / Scalar(absorber_.mass);
     return spring;
   }
-  /// Sets the entries of the Jacobian that are zero without the spring.
   template <class Set>
   void spring_jacobian(Set&& set) const {
     const int own = first_state(chain_.loaded_node());
@@ -321,7 +321,7 @@ class BasicCableElements {
   std::vector<Matrix<Real, 2>> bar_damping_;  // β k_e at rest, per bar
 };
 
-/// The cable elements with numbers of type `double`.
+/// The equations of motion BasicCableElements with numbers of type `double`.
 using CableElements = BasicCableElements<double>;
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

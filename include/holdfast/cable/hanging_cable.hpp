@@ -9,28 +9,28 @@
 
 namespace holdfast {
 
-/// Horizontal and vertical extent of a segment of an elastic catenary.
+/// Horizontal and vertical extent of a segment of an elastic catenary, as functions of its
+/// horizontal tension H (N) and of the upward force V (N) on its left end.
 template <class Scalar>
 struct CatenaryExtent {
   Scalar horizontal;             ///< horizontal extent (m)
   Scalar vertical;               ///< vertical extent (m), downward positive
-  Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V), forces at the left end (m/N)
+  Matrix<Scalar, 2> derivative;  ///< derivative matrix ∂(horizontal, vertical)/∂(H, V) (m/N)
 };
 
-/// The extent x, y (m) of a segment of an elastic catenary of unstretched length l. w is its weight
-/// (N per unstretched metre), EA its axial stiffness, H its horizontal tension, V the upward force
-/// on its left end. At the unstretched coordinate s the tension is T(s) = √(H² + (V − w s)²):
+/// Horizontal extent x and downward extent y (m) of a segment of an elastic catenary. The tension
+/// is T(s) = √(H² + (V − w s)²) at the coordinate s, the unstretched length from the left end:
 ///
 ///     x = H l/EA + (H/w) [asinh(V/H) − asinh((V − w l)/H)]
 ///     y = l (2V − w l)/(2EA) + [T(0) − T(l)]/w
 ///
 /// The derivative of (x, y) by (H, V) is the Hessian of the complementary energy ∫ (T²/2EA + T) ds:
 /// symmetric, positive definite for H > 0. Source: H. M. Irvine, Cable Structures, 1981, Sect. 1.4.
-/// @param weight          w (N/m), > 0
-/// @param stiffness       EA (N), > 0
-/// @param tension         H (N), > 0
-/// @param vertical_force  V (N), of either sign
-/// @param length          l (m), ≥ 0
+/// @param weight          weight w per unstretched length (N/m), > 0
+/// @param stiffness       axial stiffness EA (N), > 0
+/// @param tension         horizontal tension H (N), > 0
+/// @param vertical_force  vertical force V (N) on the left end, upward positive
+/// @param length          unstretched length l (m) of the segment, ≥ 0
 template <class Scalar>
 CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiffness,
                                        const Scalar& tension, const Scalar& vertical_force,
@@ -51,9 +51,9 @@ CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiff
   return extent;
 }
 
-/// Outcome of the search for an equilibrium.
+/// Outcome of the search for the equilibrium of a cable of span L.
 enum class EquilibriumOutcome {
-  converged,  ///< bars: forces balance to round-off; catenary: ends within 2·10⁻¹¹ L of supports
+  converged,  ///< bars: forces balanced to round-off; catenary: ends within 2·10⁻¹¹ L of supports
   not_converged,  ///< no equilibrium found: slack bars, or a load too large for the precision
 };
 
@@ -67,15 +67,16 @@ struct LoadedCable {
 
 /// The exact statics of an elastic cable: two elastic catenaries, joined at the point load.
 ///
-/// The unstretched length l₀ follows from the sag of the bare cable, that is, under its own weight.
-/// Across a downward load P (N) the vertical force in the cable drops by P. Where the right end
-/// lies on its support (L, 0), the energy ∫ (T²/2EA + T) ds − H L is stationary in (H, V). It is
-/// strictly convex: every load has exactly one solution, and Newton's method with backtracking
-/// finds it from any start. Source: H. M. Irvine, Cable Structures, 1981, Sect. 1.4.
+/// The bare cable carries its own weight only; its sag determines the unstretched length l₀. A
+/// material point has the coordinate s (m), 0 … l₀: the unstretched length from the left support.
+/// The load P (N, downward positive) acts at s_p, the parameter `place`. In equilibrium the right
+/// end lies on its support (L, 0), and the strictly convex energy ∫ (T²/2EA + T) ds − H L is
+/// stationary in (H, V). Every load has exactly one solution, found by Newton's method with
+/// backtracking from any start. Source: H. M. Irvine, Cable Structures, 1981, Sect. 1.4.
 template <class Scalar>
 class HangingCable {
  public:
-  /// Computes the bare cable. @param conductor  conductor of the cable, one that `validate` accepts
+  /// Computes the bare cable. @param conductor  admissible conductor, see `validate`
   explicit HangingCable(const Conductor<Scalar>& conductor)
       : weight_(conductor.weight_per_length()),
         stiffness_(conductor.axial_stiffness()),
@@ -99,7 +100,7 @@ class HangingCable {
     return {bare_tension_, weight_ * length_ / Scalar(2), bare_outcome_};
   }
 
-  /// Unstretched coordinate s (m, from the left) of the material point at x (m) in the bare cable.
+  /// Coordinate s (m) of the material point that lies at x (m, 0 … L) in the bare cable.
   Scalar material_coordinate(const Scalar& x) const {
     using std::abs;
     Scalar below(0), above = length_, s = length_ * x / span_;
@@ -114,7 +115,7 @@ class HangingCable {
     return s;
   }
 
-  /// Equilibrium under any load P (N, downward) at unstretched coordinate s_p (m), 0 < s_p < l₀.
+  /// Equilibrium under any load P (N) at the coordinate s_p = `place` (m), 0 < s_p < l₀.
   LoadedCable<Scalar> under_load(const Scalar& load, const Scalar& place) const {
     LoadedCable<Scalar> cable = bare();
     cable.vertical_force += load * (Scalar(1) - place / length_);
@@ -148,7 +149,7 @@ class HangingCable {
     return {none, none, EquilibriumOutcome::not_converged};
   }
 
-  /// Extent (m) of the whole cable with the forces H, V of `cable` and a load P (N) at s_p (m).
+  /// Extent of the whole cable with the forces H and V of `cable` and a load P (N) at s_p (m).
   CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
                                const Scalar& place) const {
     const auto left = extent(cable, place);
@@ -159,12 +160,12 @@ class HangingCable {
             left.derivative + right.derivative};
   }
 
-  /// Extent (m) from the left support to the material point s (m), left of the load: 0 ≤ s ≤ s_p.
+  /// Extent from the left support to a material point s (m) left of the load, 0 ≤ s ≤ s_p.
   CatenaryExtent<Scalar> extent(const LoadedCable<Scalar>& cable, const Scalar& s) const {
     return catenary_extent<Scalar>(weight_, stiffness_, cable.tension, cable.vertical_force, s);
   }
 
-  /// Position [x, drop] (m) of the material point s (m), 0 ≤ s ≤ l₀, with a load P (N) at s_p (m).
+  /// Position [x, y] (m), y downward, of the material point s (m), 0 … l₀, with a load P at s_p.
   Vector<Scalar, 2> point(const LoadedCable<Scalar>& cable, const Scalar& load, const Scalar& place,
                           const Scalar& s) const {
     const auto left = extent(cable, s < place ? s : place);
@@ -226,25 +227,24 @@ class HangingCable {
   EquilibriumOutcome bare_outcome_ = EquilibriumOutcome::not_converged;
 };
 
-/// Force–displacement relation of the loaded point of a cable by the exact statics.
-///
-/// The interface equals that of `IrvinePointLoad`; the displacement w is measured from the bare
-/// cable. Results are NaN where `HangingCable::under_load` finds no equilibrium.
+/// Force–displacement relation of the loaded point of a cable by the exact statics of HangingCable.
+/// The interface equals that of `IrvinePointLoad`. Load P and displacement w are downward positive;
+/// w is measured from the cable without load. Results are NaN if no equilibrium is found.
 template <class Scalar>
 class CatenaryPointLoad {
  public:
   /// @param conductor  conductor of the cable, one that `validate` accepts
-  /// @param position   distance x_p (m) of the loaded material point from the left support in the
-  ///                   bare cable, inside the span
+  /// @param position   horizontal distance x_p (m) of the loaded point from the left support in the
+  ///                   cable without load, 0 < x_p < span
   CatenaryPointLoad(const Conductor<Scalar>& conductor, const Scalar& position)
       : cable_(conductor),
         place_(cable_.material_coordinate(position)),
         bare_drop_(cable_.extent(cable_.bare(), place_).vertical),
         lowest_load_(-conductor.weight() / Scalar(2)) {}
 
-  /// The cable's exact statics for any load and place.
+  /// The cable's exact statics, for any load at any point.
   const HangingCable<Scalar>& cable() const { return cable_; }
-  /// Unstretched coordinate s_p (m) of the loaded point.
+  /// Unstretched length s_p (m) of the cable from the left support to the loaded point.
   const Scalar& material_coordinate() const { return place_; }
 
   /// Horizontal tension H (N) under a load P (N).
@@ -255,7 +255,7 @@ class CatenaryPointLoad {
     return cable_.extent(cable_.under_load(load, place_), place_).vertical - bare_drop_;
   }
 
-  /// Displacement (m), under a load P (N), of the point that hangs at x (m) in the bare cable.
+  /// Displacement (m), under a load P (N), of the point that lies at x (m, 0 … L) without load.
   Scalar deflection(const Scalar& x, const Scalar& load) const {
     const Scalar s = cable_.material_coordinate(x);
     const auto loaded = cable_.under_load(load, place_);
@@ -272,7 +272,7 @@ class CatenaryPointLoad {
     return Scalar(1) / left.row(1).dot(change);
   }
 
-  /// Load −μ g L/2 (N), the lower limit of `IrvinePointLoad`; this class is valid for any load.
+  /// Lower limit −μ g L/2 (N) of the load of `IrvinePointLoad`; this class itself has no limit.
   Scalar lowest_load() const { return lowest_load_; }
 
  private:

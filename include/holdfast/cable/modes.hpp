@@ -17,13 +17,13 @@ enum class ModeFamily {
 
 /// One in-plane mode of a shallow cable.
 struct CableMode {
-  ModeFamily family;               ///< symmetry, which decides the formula of the shape
+  ModeFamily family;               ///< symmetry of the mode, see shape()
   double dimensionless_frequency;  ///< dimensionless frequency ω̄ = ω L/√(H/μ), > 0
   double frequency;                ///< natural frequency ω/2π (Hz)
 
-  /// Shape at x̂ = x/L, 0 … 1, with largest magnitude near 1: sin(ω̄ x̂) of an antisymmetric mode,
-  /// [cos(ω̄/2) − cos(ω̄/2 − ω̄ x̂)]/(1 + |cos(ω̄/2)|) of a symmetric one. This is Irvine's shape,
-  /// scaled so that it is finite at cos(ω̄/2) = 0 too, the case of the taut string.
+  /// Vertical shape at `place` x̂ = x/L, 0 … 1, with largest magnitude near 1: sin(ω̄ x̂) of an
+  /// antisymmetric mode, [cos(ω̄/2) − cos(ω̄/2 − ω̄ x̂)]/(1 + |cos(ω̄/2)|) of a symmetric one. The
+  /// latter is Irvine's shape, scaled to be finite at cos(ω̄/2) = 0 too, the case of a taut string.
   double shape(double place) const {
     if (family == ModeFamily::antisymmetric) return std::sin(dimensionless_frequency * place);
     const double half = dimensionless_frequency / 2, at_support = std::cos(half);
@@ -32,13 +32,12 @@ struct CableMode {
   }
 };
 
-/// The dimensionless frequency ω̄ of the n-th symmetric mode, n ≥ 1, for Irvine's parameter λ² > 0.
-/// It is the root, with y = ω̄/2, of
+/// The dimensionless frequency ω̄ = ω L/√(H/μ) of the n-th symmetric mode, n ≥ 1, for Irvine's
+/// parameter λ² > 0. With y = ω̄/2 it is the root between (n − 1/2) π and (n + 1/2) π of
 ///
 ///     tan y = y − (4/λ²) y³.
 ///
-/// Multiplied by cos y, the equation has no pole, and its residual has opposite signs at y = (n ∓
-/// 1/2) π. Bisection between these points solves it for every λ² > 0. Source: H. M. Irvine, T. K.
+/// Bisection finds it for every λ² > 0 from the equation times cos y. Source: H. M. Irvine, T. K.
 /// Caughey, The linear theory of free vibrations of a suspended cable, Proc. R. Soc. A 341 (1974).
 template <class Scalar>
 Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
@@ -56,8 +55,8 @@ Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
   }
 }
 
-/// The `count` lowest in-plane modes in ascending order of frequency. At a crossover
-/// (two equal frequencies) the symmetric mode comes first.
+/// The `count` lowest in-plane modes of a conductor as a shallow cable (Irvine's linear theory), in
+/// ascending order of frequency. Of two equal frequencies the symmetric mode comes first.
 /// @throws InvalidParameter for an inadmissible conductor, or a count outside 1 … 10⁵
 inline std::vector<CableMode> irvine_modes(const Conductor<double>& conductor, int count) {
   validate(conductor);

@@ -13,15 +13,15 @@
 namespace holdfast {
 
 /// Irvine's parabolic cable under one vertical point load (Kollár 2022, Eq. 1 and its cubic). A
-/// load P (N, downward) at x_p adds h (N) to the horizontal tension H. For the symbols of
+/// load P (N, downward) at x_p adds h (N) to the horizontal tension H. With the symbols of
 /// `Conductor` and x̂ = x/L, x̂_p = x_p/L, P̂ = P/(μ g L), ĥ = h/H:
 ///
 ///     ĥ³ + (2 + λ²/24) ĥ² + (1 + λ²/12) ĥ − (λ²/2) x̂_p (1 − x̂_p) P̂ (1 + P̂) = 0
 ///     w(x) = μ g L²/(H (1 + ĥ)) [ P̂ x̂_< (1 − x̂_>) − (ĥ/2) x̂ (1 − x̂) ],
 ///
-/// x̂_<, x̂_> are the smaller and the larger of x̂ and x̂_p; w is the displacement from the bare cable.
-/// The equations hold for small slopes (f/L up to about 1/8) and P̂ > −1/2; for P̂ < −1/2 the cubic's
-/// ĥ rises again. Source: H. M. Irvine, Cable Structures, MIT Press, 1981, Sect. 2.4.
+/// x̂_<, x̂_> are the smaller and the larger of x̂ and x̂_p. w (m) is the displacement (downward)
+/// from the cable without load. The equations are valid for small slopes, f/L up to about 1/8, and
+/// P̂ > −1/2; below, ĥ would rise again. Source: H. M. Irvine, Cable Structures, 1981, Sect. 2.4.
 template <class Scalar>
 class IrvinePointLoad {
  public:
@@ -34,10 +34,8 @@ class IrvinePointLoad {
         parameter_(conductor.irvine_parameter()),
         place_(position / conductor.span) {}
 
-  /// The relative additional tension ĥ = h/H, the only root > −1 of the cubic, at P > −μ g L/2 (N).
-  ///
-  /// The cubic is negative at ĥ = −1 and convex where it rises, so that Newton's method started
-  /// right of the root converges monotonically.
+  /// Relative additional tension ĥ = h/H under a load P > −μ g L/2 (N): the only root > −1 of the
+  /// cubic, by Newton's method from the right, which converges monotonically.
   Scalar relative_additional_tension(const Scalar& load) const {
     const Scalar relative = load / weight_;
     const Scalar a = Scalar(2) + parameter_ / Scalar(24), b = Scalar(1) + parameter_ / Scalar(12);
@@ -59,7 +57,7 @@ class IrvinePointLoad {
     return tension_ * (Scalar(1) + relative_additional_tension(load));
   }
 
-  /// Displacement w(x) (m) in the direction of the load P (N) that causes it, x (m) = 0 … L.
+  /// Downward displacement w(x) (m) of the cable at x = 0 … L (m) under a load P (N).
   Scalar deflection(const Scalar& x, const Scalar& load) const {
     const Scalar at = x / span_, added = relative_additional_tension(load);
     const Scalar lower = at < place_ ? at : place_, upper = at < place_ ? place_ : at;
@@ -68,7 +66,7 @@ class IrvinePointLoad {
             added / Scalar(2) * at * (Scalar(1) - at));
   }
 
-  /// Displacement w(x_p) (m) of the loaded point under a load P (N).
+  /// Downward displacement w(x_p) (m) of the loaded point under a load P (N).
   Scalar displacement(const Scalar& load) const { return deflection(place_ * span_, load); }
 
   /// Tangent stiffness dP/dw (N/m) of the loaded point at a load P (N).
@@ -86,7 +84,7 @@ class IrvinePointLoad {
     return weight_ / (scale() * form * rate);
   }
 
-  /// Load −μ g L/2 (N), at and below which the equations of this class are not valid.
+  /// Lower limit −μ g L/2 (N) of the load: the equations of this class are valid only above it.
   Scalar lowest_load() const { return -weight_ / Scalar(2); }
 
  private:
@@ -95,39 +93,39 @@ class IrvinePointLoad {
   Scalar tension_, weight_, span_, parameter_, place_;
 };
 
-/// Force–displacement relation of the cable at the absorber's place. Both are downward positive and
-/// measured from the equilibrium with the absorber's weight, as in Kollár 2022, Fig. 2.
+/// Force–displacement relation of the cable at the absorber. Force F (N) and displacement w (m) are
+/// downward positive. F is added to the absorber's weight, and w is measured from the equilibrium
+/// under this weight, as in Kollár 2022, Fig. 2.
 /// @tparam PointLoad  `IrvinePointLoad<double>` (parabola) or `CatenaryPointLoad<double>` (exact)
 template <class PointLoad>
 class StaticsFromRest {
  public:
-  /// @param model         relation of load and displacement, measured from the bare cable
+  /// @param model         force–displacement relation measured from the cable without absorber
   /// @param resting_load  weight of the absorber (N), ≥ 0
   StaticsFromRest(PointLoad model, double resting_load)
       : model_(std::move(model)),
         resting_load_(resting_load),
         resting_displacement_(model_.displacement(resting_load)) {}
 
-  /// Force–displacement relation with load and displacement measured from the bare cable.
+  /// Force–displacement relation measured from the cable without absorber.
   const PointLoad& model() const { return model_; }
 
-  /// Drop (m) of the absorber's place from the bare cable to the equilibrium.
+  /// Downward displacement (m) of the cable at the absorber under the absorber's weight alone.
   double resting_displacement() const { return resting_displacement_; }
 
-  /// Horizontal tension H + h (N) under a force (N) in addition to the absorber's weight.
+  /// Horizontal tension (N) of the cable under the absorber's weight and a force F (N).
   double tension(double force) const { return model_.tension(resting_load_ + force); }
 
-  /// Displacement w (m) under a force (N) > lowest_force() in addition to the absorber's weight.
+  /// Displacement w (m) from the equilibrium under a force F (N) > lowest_force().
   double displacement(double force) const {
     return model_.displacement(resting_load_ + force) - resting_displacement_;
   }
 
-  /// Tangent stiffness dF/dw (N/m) at a force F (N) in addition to the absorber's weight.
+  /// Tangent stiffness dF/dw (N/m) at a force F (N) > lowest_force().
   double stiffness(double force) const { return model_.stiffness(resting_load_ + force); }
 
-  /// Force F (N) that displaces the absorber's place by w (m), by Newton's method on the increasing
-  /// w(F) within a bracket.
-  /// @throws InvalidParameter for a w that is not finite or needs an F not above lowest_force()
+  /// Force F (N) that causes a displacement w (m) at the absorber, by Newton's method in a bracket.
+  /// @throws InvalidParameter if w is not finite or would need a force F ≤ lowest_force()
   double force(double displacement_sought) const {
     require_finite("displacement", displacement_sought, "m");
     const double floor = lowest_force() * (1.0 - 1e-9);
@@ -148,8 +146,8 @@ class StaticsFromRest {
     return guess;
   }
 
-  /// Lower limit (N) of the force in addition to the absorber's weight. At this limit the force and
-  /// the weight together pull up with half the cable's weight, the limit of `IrvinePointLoad`.
+  /// Lower limit (N) of the force F, negative. At this limit F and the absorber's weight together
+  /// pull the cable up with half of the cable's weight, see `IrvinePointLoad`.
   double lowest_force() const { return model_.lowest_load() - resting_load_; }
 
  private:
@@ -179,14 +177,15 @@ StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// Method that linearises the cable's force F(w) over the displacement w (Kollár 2022, Eq. 2).
+/// Definition of the stiffness k₁ of the cable's nonlinear force F(w) over the displacement w, see
+/// conductor_stiffness(). `below` and `above` are the members of ReadingRange.
 enum class StiffnessReading {
-  tangent,  ///< slope at the equilibrium with the absorber's weight
-  secant,   ///< slope of the chord over ReadingRange, (F(below) − F(−above))/(below + above)
+  tangent,        ///< slope dF/dw at w = 0, the equilibrium with the absorber's weight
+  secant,         ///< secant slope over the range, (F(below) − F(−above))/(below + above)
   least_squares,  ///< slope of the least-squares line of F(w), −above ≤ w ≤ below
 };
 
-/// Displacements (m) from the equilibrium with the absorber's weight over which k₁ is determined.
+/// Range of displacements (m) from the equilibrium with the absorber's weight, −above … below.
 struct ReadingRange {
   double below;  ///< largest displacement downward (m), ≥ 0
   double above;  ///< largest displacement upward (m), ≥ 0
@@ -215,10 +214,10 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 
 }  // namespace detail
 
-/// The conductor's stiffness k₁ = ΔP/Δw (N/m) at the absorber's place (Kollár 2022, Eq. 2).
-/// @param statics  force–displacement relation at that place
-/// @param reading  method; the least-squares line need not pass through the equilibrium
-/// @param range    displacements over which k₁ is determined; StiffnessReading::tangent ignores it
+/// The conductor's linear stiffness k₁ (N/m) at the absorber (Kollár 2022, Eq. 2).
+/// @param statics  force–displacement relation at the absorber, a StaticsFromRest
+/// @param reading  definition of k₁; the least-squares line need not pass through the equilibrium
+/// @param range    displacements over which k₁ is determined, unused for StiffnessReading::tangent
 /// @throws InvalidParameter for a negative or empty range, or one with a force ≤ lowest_force()
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,

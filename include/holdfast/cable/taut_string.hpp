@@ -42,7 +42,7 @@ struct TautString {
   }
 };
 
-/// Refuses a string outside the ranges that its members state.
+/// Rejects a string with a member outside the range stated there.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const TautString<double>& string) {
   require_positive("tension T", string.tension, "N");
@@ -61,11 +61,11 @@ TautString<Scalar> taut_string(const Conductor<Scalar>& conductor) {
 }
 
 /// The receptance H(s) = sinh(s a/c) sinh(s (L − a)/c) / (s Z_c sinh(s L/c)) (m/N) of the string at
-/// a place a, for all its modes; c is the wave speed, Z_c the wave impedance and L the span.
-/// Decaying exponentials avoid overflow for Re s ≥ 0. The arguments are not checked.
+/// the distance a from its left support. It includes all modes. c is the wave speed, Z_c the wave
+/// impedance and L the span. The arguments are not checked.
 /// @param string  the string; its damping and bending stiffness are ignored
 /// @param place   distance a (m) from the left support, inside the span
-/// @param s       complex frequency (1/s), Re s ≥ 0, not the pole of a mode
+/// @param s       complex frequency (1/s) with Re s ≥ 0; neither 0 nor a pole ± iω of a mode
 template <class Scalar>
 std::complex<Scalar> receptance(const TautString<Scalar>& string, const Scalar& place,
                                 const std::complex<Scalar>& s) {
@@ -76,9 +76,9 @@ std::complex<Scalar> receptance(const TautString<Scalar>& string, const Scalar& 
          (Scalar(2) * s * string.wave_impedance() * left_behind(string.span));
 }
 
-/// The modes sin(nπx/L), n = 1 … count, with their shapes at a place a (m) from the left support.
-/// @throws InvalidParameter for an inadmissible string, a place outside it or a count outside
-///         1 … 10⁴
+/// The modes sin(nπx/L), n = 1 … `count`, with their shapes at x = `place` (m), measured from the
+/// left support.
+/// @throws InvalidParameter for a string, place (inside the span) or count (1 … 10⁴) out of range
 template <class Scalar>
 std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, const Scalar& place,
                                             int count) {
@@ -95,16 +95,15 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
   return modes;
 }
 
-/// An infinitely long string with a clamp, as one mode. Its receptance H(s) (m/N) satisfies 1/H = 2
-/// Z_c s + M s² + k with Z_c = √(T μ). No waves return from the ends of the string.
+/// An infinitely long string with a clamp, represented by one mode: no wave returns from the ends.
+/// The receptance H (m/N) at the complex frequency s satisfies 1/H(s) = 2 Z_c s + M s² + k.
 ///
-/// A mode needs a stiffness k and a mass M, which an infinite string without clamp lacks. Both are
-/// chosen so small that they change only the thirteenth digit: k = 10⁻¹³ · 2 Z_c/τ has the time
-/// constant 10¹³ τ, and M is at least 10⁻¹³ · 2 Z_c τ. With this least mass the velocity follows a
-/// force within far less than τ, so that it is settled when the computer samples it.
-/// @param wave_impedance   Z_c (N s/m), > 0
-/// @param clamp_mass       M (kg) of the clamp, ≥ 0
-/// @param sampling_period  τ (s), > 0
+/// A mode needs a stiffness k and a mass M > 0, which an infinite string without clamp lacks. Hence
+/// k = 10⁻¹³ · 2 Z_c/τ, and M is at least 10⁻¹³ · 2 Z_c τ. These values are so small that they only
+/// change the thirteenth digit. With the least M the velocity follows a force in far less than τ.
+/// @param wave_impedance   wave impedance Z_c = √(T μ) (N s/m) of the string, > 0
+/// @param clamp_mass       mass M (kg) of the clamp, ≥ 0
+/// @param sampling_period  sampling period τ (s), > 0
 /// @throws InvalidParameter outside these ranges
 inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clamp_mass,
                                               double sampling_period) {
@@ -118,19 +117,20 @@ inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clam
 }
 
 /// A reduced set of modes of the string, accurate below the frequency of mode `count`. It contains
-/// the modes 1 … count. The higher modes, up to the frequency `highest`, are combined in bundles of
-/// increasing size. A bundle that begins with mode n has h = 1 + (n − count − 1)/10 modes, rounded
-/// down, and fewer with bending stiffness.
+/// the modes 1 … `count`. The higher modes, up to the frequency `highest`, are combined in bundles
+/// of increasing size. A bundle that begins with mode n combines h = 1 + (n − count − 1)/10 modes,
+/// rounded down, and fewer with bending stiffness.
 ///
-/// A bundle of h modes is one mode of mass M = μL/(2h); its φ² is the mean φ² of its modes. With
-/// the frequency ω = √(ω(n − ½) ω(n + h − ½)) its static deflection is nearly that of its h modes.
-/// Its damping ratio is about half its relative bandwidth, so that no waves return to the place a.
-/// Without bundles the string would act at high frequencies like a mass 1/Σ(φ²/M) at the place.
+/// The set contains one mode in place of each bundle. Its modal mass is M = μL/(2h), and the square
+/// φ² of its shape at `place` is the mean φ² of the h modes. With its angular frequency
+/// √(ω(n − ½) ω(n + h − ½)), its static deflection is nearly that of the h modes. Its damping ratio
+/// is about half its relative bandwidth, so that no waves return to `place`. Without bundles the
+/// string would act there at high frequencies like a mass 1/Σ(φ²/M).
 /// @param string   string whose modes are bundled
-/// @param place    distance a (m) from the left support, inside the span
+/// @param place    distance (m) from the left support, inside the span
 /// @param count    number of modes that are not bundled, 1 … 10⁴
-/// @param highest  highest ω (rad/s) of the bundles; no bundles if mode count + 1 is not below it
-/// @throws InvalidParameter in the cases of `string_modes`, and for a frequency that is not finite
+/// @param highest  upper limit (rad/s) of the angular frequency of a mode that begins a bundle
+/// @throws InvalidParameter in the cases of `string_modes`, or if `highest` is not finite
 template <class Scalar>
 std::vector<PlaceMode<Scalar>> bundled_string_modes(const TautString<Scalar>& string,
                                                     const Scalar& place, int count,

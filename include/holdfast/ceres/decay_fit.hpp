@@ -18,14 +18,13 @@
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
-/// Fits of the plant to decay records; this header needs the package Ceres Solver.
+/// Fits of a plant to records of its free decay; this header needs the package Ceres Solver.
 namespace holdfast::fit {
 
 namespace detail {
 
 using Theta = std::array<double, unknowns>;
 
-/// The result of one run of Ceres.
 struct DecayRun {
   bool at_minimum;  // inside the admissible range, converged
   Theta theta;
@@ -112,8 +111,7 @@ inline DecayRun run_from(const DecayResiduals& residuals, const DecayFitOptions&
   return run;
 }
 
-/// The standard deviation of residuals r with Gaussian noise, estimated by 1.4826 times the median
-/// of |r|, on which a few outliers have little effect.
+/// Robust estimate of the standard deviation of residuals r: 1.4826 times the median of |r|.
 inline double median_deviation(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
   for (double& size : sizes) size = std::abs(size);
@@ -176,8 +174,7 @@ inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayFitOp
   return minimum;
 }
 
-/// Whether the record determines the minimum: at least one parameter is not below its standard
-/// error. Otherwise the cost is so flat that the solver stops at an arbitrary point.
+/// Whether a parameter is at least its standard error; else the cost is too flat for a minimum.
 inline bool is_determined(const DecayMinimum& minimum, const DecayFitOptions& fit_options) {
   for (std::size_t k = 0; k < fit_options.free.size(); ++k)
     if (minimum.standard_errors[k] <= parameter_of(minimum.plant, fit_options.free[k])) return true;
@@ -278,19 +275,20 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 
 }  // namespace detail
 
-/// Fits the plant's free decay from rest at z₁ = z₂ = z₀ to a record of z₁. If the absorber's
-/// damping c₂ is fitted, the fit starts from several values of c₂ and reports all minima: a heavily
-/// and a lightly damped absorber often fit the same record.
+/// Fits parameters of a plant to a record of the conductor's displacement z₁ in a free decay. The
+/// decay starts from rest at z₁ = z₂ = z₀, where z₂ is the absorber's displacement. If the damping
+/// c₂ of the absorber is fitted, the fit starts from several values of c₂ and reports all minima: a
+/// heavily and a lightly damped absorber often fit the same record.
 ///
 /// The unknowns are the logarithms of the parameters. Each parameter stays within a factor 10⁶ of a
 /// reference: its value in `plant`, but the critical damping 2 √(k₂m₂) for c₂ and the record's
 /// first z₁ for z₀. Derivatives are exact (dual numbers).
-/// @param record       at least 8 ascending instants; z₁ ≠ 0 at the first one
-/// @param plant        start values of the fitted parameters, and fixed values of all others
+/// @param record       finite z₁ at 8 or more ascending instants; z₁ ≠ 0 at the first one
+/// @param plant        start values of fitted parameters other than c₂; values of all others
 /// @param fit_options  parameters that are fitted, and quantities of the record to be matched
-/// @throws InvalidParameter for an inadmissible plant; a record with fewer instants, not ascending,
-///         not finite, or with z₁ = 0 at its first instant; no fitted parameter, one listed twice,
-///         one other than c₂ that starts from 0, or not fewer fitted parameters than measures
+/// @throws InvalidParameter for an inadmissible plant or record; if no parameter is fitted, one is
+///         listed twice, or one other than c₂ starts from 0; for a target of measures (DecayTarget)
+///         also unless there are fewer fitted parameters than measures
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
                           const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);

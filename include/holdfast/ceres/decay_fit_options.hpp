@@ -4,10 +4,10 @@
 
 #include "holdfast/plant/two_mass.hpp"
 
-/// Options and results of a fit to a decay record; this header needs no Ceres.
+/// Options and results of a fit to a free-decay record; this header does not need Ceres Solver.
 namespace holdfast::fit {
 
-/// A parameter of the plant that a fit may determine; m₂ is known from the absorber's design.
+/// A parameter of the plant that can be fitted. The absorber's mass m₂ is taken as known.
 enum class PlantParameter {
   conductor_mass,       ///< mass m₁ (kg) of the conductor
   conductor_stiffness,  ///< stiffness k₁ (N/m) of the conductor
@@ -25,11 +25,11 @@ inline double parameter_of(const TwoMass<double>& plant, PlantParameter paramete
   return plant.*members[static_cast<int>(parameter)];
 }
 
-/// Quantities of a record to which the plant is fitted.
+/// Errors that a fit minimises. The first two targets are targets of measures, see DecayMeasures.
 enum class DecayTarget {
   first_peak_and_period,            ///< relative errors of first peak and period
   first_peak_period_and_decrement,  ///< relative errors of peak, period and log. decrement
-  time_history,                     ///< errors of z₁ at every instant
+  time_history,                     ///< errors of the conductor's displacement z₁ at each instant
 };
 
 /// Whether a target consists of measures (peak, period, decrement), not of the time history.
@@ -39,24 +39,24 @@ inline bool is_measured(DecayTarget target) { return target != DecayTarget::time
 struct DecayFitOptions {
   /// Parameters that are fitted, each listed once.
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};
-  DecayTarget target = DecayTarget::time_history;  ///< quantities of the record to be matched
-  /// Whether Huber's loss limits outliers (time history only). Its scale is 1.345 standard
-  /// deviations, estimated from the median |residual| (95 % efficient for Gaussian noise).
+  DecayTarget target = DecayTarget::time_history;  ///< errors that the fit minimises
+  /// Whether Huber's loss limits the effect of outliers (time history only). Its scale is 1.345
+  /// standard deviations, estimated from the median |residual| (95 % efficient for Gaussian noise).
   bool robust = true;
-  /// Whether the initial displacement z₀ is fitted too (time history only), as a measured record
-  /// requires. Otherwise z₀ is the record's first value, which is exact in a computed record.
+  /// Whether the initial displacement z₀ is fitted too (time history only); advisable for measured
+  /// records. Otherwise z₀ is the record's first value, which is exact in a computed record.
   bool fit_initial_displacement = true;
 };
 
-/// One local minimum of the misfit.
+/// One local minimum of the cost of a fit.
 struct DecayMinimum {
-  TwoMass<double> plant;        ///< the given plant with the values found for fitted parameters
+  TwoMass<double> plant;        ///< the given plant with the fitted values of its free parameters
   double initial_displacement;  ///< initial displacement z₀ (m)
-  /// Standard errors of the fitted parameters, ordered as DecayFitOptions::free. They follow from
-  /// the scatter of the residuals, which for measures is taken as at least 1 %. With a robust loss
-  /// they follow from Huber's covariance formula (Robust Statistics, 1981, Sect. 7.6).
+  /// Standard errors of the fitted parameters, in their units, ordered as DecayFitOptions::free.
+  /// They follow from the scatter of the residuals: for measures at least 1 %, for a time history
+  /// by Huber's covariance formula (Robust Statistics, 1981, Sect. 7.6).
   std::vector<double> standard_errors;
-  double residual;  ///< root mean square residual: in m for the time history, else relative
+  double residual;  ///< root mean square error: in m for a time history, else relative
   /// Cost ½ Σ loss(residual), dimensionless; the loss is the square or Huber's. Residuals of a time
   /// history are relative to the record's first |z₁|.
   double cost;
@@ -65,18 +65,19 @@ struct DecayMinimum {
 
 /// Outcome of a fit.
 enum class FitOutcome {
-  converged,  ///< at least one start led to a minimum
-  /// Every start ran to the edge of the admissible range, could not be evaluated, or ended where
-  /// the standard errors of all fitted parameters exceed their values.
+  converged,  ///< the fit found a minimum from at least one start value
+  /// From every start the fit failed, ran to the edge of the admissible range, or ended where all
+  /// fitted parameters are smaller than their standard errors; or DecayFit::starts is 0.
   no_minimum,
 };
 
-/// Result of a fit: the minima found from several start values (`starts`).
+/// Result of fit_decay(): the minima found from one or several start values.
 struct DecayFit {
   FitOutcome outcome;                ///< whether a minimum was found
   std::vector<DecayMinimum> minima;  ///< minima found, the deepest first
-  int starts;  ///< number of starts: 8 where c₂ is fitted, else 1; 0 for a target of measures where
-               ///< the record has fewer than four peaks
+  /// Number of start values: 8 if c₂ is fitted, else 1; 0 if the target consists of measures and
+  /// the record has fewer than four peaks.
+  int starts;
 };
 
 }  // namespace holdfast::fit

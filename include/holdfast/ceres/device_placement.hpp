@@ -13,7 +13,7 @@
 #include "holdfast/ceres/device_placement_options.hpp"
 #include "holdfast/core/errors.hpp"
 
-/// Search for the best place and strength of a device; this header needs the package Ceres Solver.
+/// Search for a device's best position and strength; this header needs the package Ceres Solver.
 namespace holdfast::placement {
 
 namespace detail {
@@ -306,23 +306,22 @@ inline Placement answer_of(LevelQuestions& questions) {
 
 }  // namespace detail
 
-/// Searches for the values of a device at which the largest of several levels is lowest:
+/// Minimax search: finds the values of a device that minimise the largest of several levels,
 ///
 ///     min over the values of  max_k level_k(values)
 ///
-/// The maximum has kinks, and many minima as the device's place passes the nodes of the modes. The
+/// The levels are quantities to be kept low, such as the vibration amplitudes of several modes. The
 /// search starts from the best local minima of a grid and from the present values. From each start,
 /// Ceres minimises p-norms of the levels one after the other, within the bounds and by central
-/// differences. Then a direct search minimises the maximum itself. The result is the best of all
-/// points evaluated, so that it is at least as good as the present values.
-///
-/// This is a search and no proof: a minimum narrower than the grid may be missed.
-/// @param values   1 … 6 values that vary
-/// @param levels   function, called at each grid point and up to some thousand times more; an
-///                 exception from it ends the search
+/// differences. Then a direct search minimises the largest level, which is not smooth. The result
+/// is the best of all points evaluated, hence at least as good as the present values. A minimum
+/// narrower than the grid spacing may be missed.
+/// @param values   1 … 6 device values to be varied, with their bounds
+/// @param levels   function that computes the levels from the device values; it is called at each
+///                 grid point and up to some thousand times more
 /// @param options  options of the search
-/// @throws InvalidParameter for values or options outside the ranges stated at their members, and
-///         the exceptions of `levels` and `options.watch`
+/// @throws InvalidParameter for values or options outside the ranges stated at their members.
+///         Exceptions of `levels` and `options.watch` end the search and are passed on.
 inline Placement best_placement(const std::vector<MovableValue>& values, const Levels& levels,
                                 const PlacementOptions& options = {}) {
   detail::validate(values, options);
